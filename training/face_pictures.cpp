@@ -57,20 +57,31 @@ class Csv {
   std::map<std::string, std::size_t> columns_;
 };
 
-std::map<std::string, std::string> read_persons(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
-  std::map<std::string, std::string> out;
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream in(line.substr(0, line.find('#')));
-    std::string picture, person;
-    if (in >> picture >> person) out[picture] = person;
+/// The person that each file shows.
+class Persons {
+ public:
+  explicit Persons(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    if (!file) throw std::runtime_error("cannot read " + path.string());
+    for (std::string line; std::getline(file, line);) {
+      std::istringstream in(line.substr(0, line.find('#')));
+      std::string picture, person;
+      if (in >> picture >> person) persons_[picture] = person;
+    }
   }
-  return out;
-}
 
-void add_clip(const std::filesystem::path& clip, const std::filesystem::path& reference, int count,
-              std::vector<FacePicture>& out) {
+  /// @return `file` where the list does not name it
+  [[nodiscard]] std::string of(const std::string& file) const {
+    const auto found = persons_.find(file);
+    return found != persons_.end() ? found->second : file;
+  }
+
+ private:
+  std::map<std::string, std::string> persons_;
+};
+
+void add_clip(const std::filesystem::path& clip, const std::filesystem::path& reference,
+              const Persons& persons, int count, std::vector<FacePicture>& out) {
   std::vector<Shape> shapes;
   for (Csv csv(reference); csv.next();) {
     Shape shape;
@@ -83,7 +94,8 @@ void add_clip(const std::filesystem::path& clip, const std::filesystem::path& re
   for (std::size_t n = 0; n < shapes.size() && video.read(picture); ++n) {
     if (n % every != 0 || eye_distance(shapes[n]) == 0) continue;
     cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
-    out.push_back({clip.stem().string(), clip.stem().string(), grey.clone(), shapes[n]});
+    const std::string name = clip.stem().string();
+    out.push_back({name, persons.of(name), grey.clone(), shapes[n]});
   }
 }
 
@@ -91,13 +103,12 @@ void add_clip(const std::filesystem::path& clip, const std::filesystem::path& re
 
 std::vector<FacePicture> load_stills(const std::filesystem::path& folder,
                                      const std::filesystem::path& persons) {
-  const auto person_of = read_persons(persons);
+  const Persons people(persons);
   std::vector<FacePicture> out;
   for (Csv csv(folder / "faces.csv"); csv.next();) {
     FacePicture face;
     face.name = csv.text("file");
-    const auto person = person_of.find(face.name);
-    face.person = person != person_of.end() ? person->second : face.name;
+    face.person = people.of(face.name);
     face.luma = cv::imread((folder / face.name).string(), cv::IMREAD_GRAYSCALE);
     if (face.luma.empty() || !csv.read(face.landmarks)) throw std::runtime_error("bad still " + face.name);
     out.push_back(std::move(face));
@@ -106,14 +117,17 @@ std::vector<FacePicture> load_stills(const std::filesystem::path& folder,
 }
 
 std::vector<FacePicture> load_clips(const std::filesystem::path& folder,
-                                    const std::filesystem::path& reference, int per_clip) {
+                                    const std::filesystem::path& reference,
+                                    const std::filesystem::path& persons, int per_clip) {
   std::vector<std::filesystem::path> clips;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (std::filesystem::exists(reference / (entry.path().stem().string() + ".csv")))
       clips.push_back(entry.path());
   std::ranges::sort(clips);
   std::vector<FacePicture> out;
-  for (const auto& clip : clips) add_clip(clip, reference / (clip.stem().string() + ".csv"), per_clip, out);
+  const Persons people(persons);
+  for (const auto& clip : clips)
+    add_clip(clip, reference / (clip.stem().string() + ".csv"), people, per_clip, out);
   return out;
 }
 

@@ -19,13 +19,15 @@ struct FacePicture {
 };
 
 /// The stills of `folder`: faces.csv names them, with 68 landmarks each.
-/// @param persons  lines "file person" for people who have several stills; '#' begins a comment
+/// @param persons  lines "file person" for people who have several files; '#' begins a comment
 [[nodiscard]] std::vector<FacePicture> load_stills(const std::filesystem::path& folder,
                                                    const std::filesystem::path& persons);
 
 /// Pictures of each clip in `folder`, evenly spaced, with the landmarks of `reference`/CLIP.csv.
+/// @param persons  as of load_stills(); clips have no extension there
 [[nodiscard]] std::vector<FacePicture> load_clips(const std::filesystem::path& folder,
-                                                  const std::filesystem::path& reference, int per_clip);
+                                                  const std::filesystem::path& reference,
+                                                  const std::filesystem::path& persons, int per_clip);
 
 /// Generated talkers.
 [[nodiscard]] std::vector<FacePicture> load_talkers(int count);

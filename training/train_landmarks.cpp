@@ -3,7 +3,9 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "common/ibug.h"
 #include "training/belief_training.h"
@@ -15,8 +17,8 @@ namespace fbs {
 namespace {
 
 constexpr int kFolds = 5;
-constexpr int kPerClip = 30, kTalkers = 40, kTextures = 600;
-constexpr int kSamplesOfAStill = 32, kSamplesOfAnother = 3;
+constexpr int kPerClip = 10, kTalkers = 40, kTextures = 600;
+constexpr int kSamplesOfAStill = 32, kSamplesOfAnother = 12;
 constexpr int kPlacesOfAStill = 10, kPlacesOfAnother = 2;
 
 /// A fold for each person, the same in every run.
@@ -104,8 +106,13 @@ void write(const LandmarkTable& table, const std::string& path) {
 
 int run(const std::filesystem::path& shared, const std::filesystem::path& persons, const std::string& out) {
   Faces faces{load_stills(shared / "faces", persons),
-              load_clips(shared / "clips", shared / "reference", kPerClip), draw_textures(kTextures)};
-  for (FacePicture& f : load_talkers(kTalkers)) faces.others.push_back(std::move(f));
+              load_clips(shared / "clips", shared / "reference", persons, kPerClip),
+              draw_textures(kTextures)};
+  const auto add = [&](std::vector<FacePicture> more) {
+    std::ranges::move(more, std::back_inserter(faces.others));
+  };
+  add(load_clips(shared / "strangers", shared / "strangers/reference", persons, kPerClip));
+  add(load_talkers(kTalkers));
   std::vector<FacePicture> all = faces.stills;
   all.insert(all.end(), faces.others.begin(), faces.others.end());
   const auto folds = folds_of(all);
@@ -131,7 +138,9 @@ int run(const std::filesystem::path& shared, const std::filesystem::path& person
     outcomes.push_back(try_search(search, strangers, part(faces.textures, fold, true), random));
   }
   std::ofstream names(out + ".folds");
-  for (const FacePicture& f : faces.stills) names << f.name << ' ' << folds.at(f.person) << '\n';
+  std::string before;
+  for (const FacePicture& f : all)
+    if (f.name != std::exchange(before, f.name)) names << f.name << ' ' << folds.at(f.person) << '\n';
   for (int fold = 0; fold < kFolds; ++fold) {
     std::vector<const Outcomes*> others;
     for (int k = 0; k < kFolds; ++k)
@@ -153,11 +162,10 @@ int run(const std::filesystem::path& shared, const std::filesystem::path& person
 
 int main(int argc, char** argv) {
   if (argc != 4) {
-    std::cerr
-        << "usage: train_landmarks SHARED PERSONS OUT\n"
-           "SHARED has faces/, clips/ and reference/. Writes the table OUT, learned from all; OUT.0 .. "
-           "OUT.4,\n"
-           "each learned without a fifth of the people; and OUT.folds: which still is in which fifth.\n";
+    std::cerr << "usage: train_landmarks SHARED PERSONS OUT\n"
+                 "SHARED has faces/, clips/, reference/ and strangers/. Writes the table OUT, learned from\n"
+                 "all; OUT.0 .. OUT.4, each learned without a fifth of the people; and OUT.folds: which\n"
+                 "still or clip is in which fifth.\n";
     return 2;
   }
   try {
