@@ -17,21 +17,20 @@ struct Effort {
   bool solves;                           ///< for patterns; otherwise they are source pictures
   int refits;                            ///< rounds of fitting states to the blend
   std::size_t draft_pictures, pictures;  ///< most that share blend errors, in drafts and at the end
-  int landmark_rest;                     ///< pictures without a search for landmarks after each with one
 
   /// @param effort  0..kMost
   [[nodiscard]] static constexpr Effort of(int effort) {
     constexpr std::array<Effort, kMost + 1> kEfforts = {{
-        {5, false, false, 0, 3, 2, 15},
-        {5, false, false, 1, 3, 1, 7},
-        {5, false, true, 1, 3, 1, 7},
-        {5, true, true, 1, 3, 1, 3},
-        {4, true, true, 1, 3, 1, 3},
-        {3, true, true, 1, 3, 1, 0},
-        {3, true, true, 2, 3, 1, 0},
-        {3, true, true, 2, 2, 1, 0},
-        {2, true, true, 2, 1, 1, 0},
-        {1, true, true, 2, 1, 1, 0},
+        {5, false, false, 0, 3, 2},
+        {5, false, false, 1, 3, 1},
+        {5, false, true, 1, 3, 1},
+        {5, true, true, 1, 3, 1},
+        {4, true, true, 1, 3, 1},
+        {3, true, true, 1, 3, 1},
+        {3, true, true, 2, 3, 1},
+        {3, true, true, 2, 2, 1},
+        {2, true, true, 2, 1, 1},
+        {1, true, true, 2, 1, 1},
     }};
     return kEfforts[static_cast<std::size_t>(effort)];
   }

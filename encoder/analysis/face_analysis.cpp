@@ -34,8 +34,7 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
       head_(finder, start.geometry, pose_of(start.seen), first, start.eye_distance_px, !settings.live),
       features_(start.geometry, pose_of(start.seen), first, settings.descent),
       landmarks_(settings.landmark_search && !settings.track_only ? &finder.landmarks() : nullptr,
-                 start.geometry, pose_of(start.seen), view(start.first.y),
-                 Effort::of(settings.effort).landmark_rest),
+                 start.geometry, pose_of(start.seen), view(start.first.y)),
       fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}),
       workers_(std::min(start.threads, kMostStarts), start.hooks) {
   now_.pose = pose_of(start.seen);
@@ -100,12 +99,11 @@ Fit FaceAnalysis::tracked(const HeadFollow::Found& head) {
 Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
   const std::vector<FitStart> contours = PictureFit::starts_of(tracked);
   const auto given = landmarks_.by_given(tracked.pose);
-  const bool searches = landmarks_.is_due();
   constexpr std::size_t kGiven = 1, kContours = 2;  // behind the search, which takes longest
   std::vector<CoarseFit> starts(kContours + contours.size());
   const auto start_from = [&](const std::optional<Offsets>& seen) {
     if (!seen) return CoarseFit{};
-    FitStart start{tracked, kLandmarkStartCounts};
+    FitStart start{tracked, kLandmarkLips, kLandmarkCounts};
     std::copy_n(seen->begin(), feature(FeatureId::kPupilRight).first_control, start.fit.offsets.begin());
     return fit_.coarse(start);
   };
@@ -114,7 +112,7 @@ Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
       starts[k] = fit_.coarse(contours[k - kContours]);
     else if (k == kGiven)
       starts[k] = start_from(given);
-    else if (searches)
+    else
       starts[k] = start_from(landmarks_.find(view(picture.y), tracked.pose, tracked.offsets));
   });
   const BestFit best = fit_.fine(starts);

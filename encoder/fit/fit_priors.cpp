@@ -12,10 +12,10 @@ bool belongs_to(std::size_t control, FeatureId first, FeatureId last) {
          control < static_cast<std::size_t>(to.first_control) + to.control_count;
 }
 
-/// Sigma of a control point about its tracked position, eye distances.
-double sigma_of(std::size_t control) {
-  if (belongs_to(control, FeatureId::kMouthOuter, FeatureId::kMouthOuter)) return kOuterLipSigma;
-  if (belongs_to(control, FeatureId::kMouthInner, FeatureId::kMouthInner)) return kInnerLipSigma;
+/// Sigma of a control point about its place in a start, eye distances.
+double sigma_of(std::size_t control, double lips) {
+  if (belongs_to(control, FeatureId::kMouthOuter, FeatureId::kMouthOuter)) return lips * kOuterLipSigma;
+  if (belongs_to(control, FeatureId::kMouthInner, FeatureId::kMouthInner)) return lips * kInnerLipSigma;
   if (belongs_to(control, FeatureId::kBrowRight, FeatureId::kBrowLeft)) return kBrowSigma;
   if (belongs_to(control, FeatureId::kUpperLidRight, FeatureId::kUpperLidLeft)) return kLidSigma;
   return kOtherSigma;
@@ -47,12 +47,13 @@ void add_light(const Fit& start, const Fit& fit, NormalEquations& normal) {
   }
 }
 
-void add_controls(const FitColumns& columns, const Fit& start, const Fit& fit, NormalEquations& normal) {
+void add_controls(const FitColumns& columns, const FitStart& start, const Fit& fit, NormalEquations& normal) {
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (!columns.has(c)) continue;
     for (int axis = 0; axis < 2; ++axis) {
       const std::size_t k = columns.of(c) + static_cast<std::size_t>(axis);
-      normal.add_prior(k, fit.offsets[c][axis] - start.offsets[c][axis], sigma_of(c) * kUnitsPerEyeDistance);
+      normal.add_prior(k, fit.offsets[c][axis] - start.fit.offsets[c][axis],
+                       sigma_of(c, start.lips) * kUnitsPerEyeDistance);
       if (c >= kExpressionControls)
         normal.add_prior(k, fit.offsets[c][axis], rest_sigma_of(c) * kUnitsPerEyeDistance);
     }
@@ -96,9 +97,9 @@ void add_gaze(const FitColumns& columns, const Fit& fit, NormalEquations& normal
 
 }  // namespace
 
-void add_priors(const FitColumns& columns, const Fit& start, const Fit& fit, NormalEquations& normal) {
-  add_pose(start.pose, fit.pose, normal);
-  add_light(start, fit, normal);
+void add_priors(const FitColumns& columns, const FitStart& start, const Fit& fit, NormalEquations& normal) {
+  add_pose(start.fit.pose, fit.pose, normal);
+  add_light(start.fit, fit, normal);
   add_controls(columns, start, fit, normal);
   add_expression(columns, fit, normal);
   add_gaze(columns, fit, normal);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "encoder/fit/fit_priors.h"
 #include "encoder/model/pose_jacobian.h"
 
 namespace fbs {
@@ -16,6 +15,8 @@ struct Bounds {
 Bounds bounds_of(std::size_t control) {
   for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
     if (control == feature(id).first_control) return {{-kMaxGazeX, -kMaxGazeY}, {kMaxGazeX, kMaxGazeY}};
+  if (control < feature(FeatureId::kBrowRight).first_control)
+    return {glm::dvec2(-kMaxLipOffset), glm::dvec2(kMaxLipOffset)};
   const std::size_t lids = feature(FeatureId::kUpperLidRight).first_control,
                     behind = feature(FeatureId::kLowerLidRight).first_control;
   return {{-kMaxOffset, control >= lids && control < behind ? -kMaxLidRise : -kMaxOffset},
@@ -39,7 +40,7 @@ void add_step(const FitColumns& columns, const cv::Mat1d& x, Fit& fit) {
 
 /// @param start  the start of `fit`
 /// @return whether the equations could be solved
-bool descend(const Comparison& comparison, int level, const Fit& start, Fit& fit) {
+bool descend(const Comparison& comparison, int level, const FitStart& start, Fit& fit) {
   for (int i = 0; i < kStepsOfLevel[level]; ++i) {
     NormalEquations normal(comparison.columns.count());
     add_priors(comparison.columns, start, fit, normal);
@@ -56,16 +57,16 @@ bool descend(const Comparison& comparison, int level, const Fit& start, Fit& fit
 CoarseFit coarse_fit(const Comparison& comparison, const FitStart& start) {
   Fit fit = start.fit;
   for (int level = kFitLevels - 1; level > 0; --level)
-    if (!descend(comparison, level, start.fit, fit)) fit = start.fit;
-  return {start.fit, fit, start.counts * mean_difference(comparison, fit)};
+    if (!descend(comparison, level, start, fit)) fit = start.fit;
+  return {start, fit, start.counts * mean_difference(comparison, fit)};
 }
 
 BestFit fine_fit(const Comparison& comparison, std::span<const CoarseFit> starts) {
   const auto nearest = std::ranges::min_element(starts, {}, &CoarseFit::difference);
   BestFit best{nearest->fit, static_cast<std::size_t>(nearest - starts.begin())};
   if (!descend(comparison, 0, nearest->start, best.fit) ||
-      mean_difference(comparison, best.fit) >= mean_difference(comparison, nearest->start))
-    best.fit = nearest->start;
+      mean_difference(comparison, best.fit) >= mean_difference(comparison, nearest->start.fit))
+    best.fit = nearest->start.fit;
   return best;
 }
 
@@ -73,7 +74,7 @@ GaussNewtonStep gauss_newton_step(const Comparison& comparison, const Fit& start
   GaussNewtonStep out{start, 0, NormalEquations(comparison.columns.count())};
   out.difference = add_picture(comparison, 0, start, out.picture);
   NormalEquations normal = out.picture;
-  add_priors(comparison.columns, start, start, normal);
+  add_priors(comparison.columns, {start}, start, normal);
   if (const auto x = normal.solve()) add_step(comparison.columns, *x, out.fit);
   return out;
 }

@@ -5,13 +5,9 @@
 #include <span>
 
 #include "encoder/fit/comparison.h"
+#include "encoder/fit/fit_priors.h"
 
 namespace fbs {
-
-struct FitStart {
-  Fit fit;
-  double counts = 1;  ///< factor on its difference when starts are compared
-};
 
 struct BestFit {
   Fit fit;
@@ -20,7 +16,8 @@ struct BestFit {
 
 /// A start taken through the coarse levels; by default one that is never chosen.
 struct CoarseFit {
-  Fit start, fit;
+  FitStart start;
+  Fit fit;
   double difference = std::numeric_limits<double>::infinity();  ///< mean_difference(), by FitStart::counts
 };
 

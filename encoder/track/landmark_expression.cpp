@@ -6,7 +6,7 @@
 namespace fbs {
 namespace {
 
-constexpr double kFoundSigma = 0.03;  ///< of a landmark, eye distances
+constexpr double kFoundSigma = 0.02;  ///< of a landmark, eye distances
 constexpr double kLidSigma = 0.1;     ///< of a lid's control point about rest, eye distances
 
 /// Whether a landmark moves with the head only: nose and corners of the eyes.

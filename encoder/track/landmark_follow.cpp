@@ -15,12 +15,8 @@ Shape projected(const PoseProjection& projection, const HeadVertices& vertices) 
 }  // namespace
 
 LandmarkFollow::LandmarkFollow(const LandmarkSearch* search, const Geometry& geometry, const Pose& pose,
-                               const cv::Mat& first, int rest)
-    : search_(search),
-      geometry_(geometry),
-      expression_(geometry),
-      expression_by_given_(geometry),
-      rest_(rest) {
+                               const cv::Mat& first)
+    : search_(search), geometry_(geometry), expression_(geometry), expression_by_given_(geometry) {
   if (const auto found = search_landmarks(first, pose, Offsets{}))
     expression_.calibrate(*found, pose, Offsets{});
 }
@@ -32,13 +28,6 @@ std::optional<LandmarkPoints> LandmarkFollow::search_landmarks(const cv::Mat& pi
       search_->follow(picture, projected(PoseProjection(pose), skinned(geometry_, before)));
   if (found.belief < FaceFinder::kBelieved) return std::nullopt;
   return found.points;
-}
-
-bool LandmarkFollow::is_due() {
-  if (search_ == nullptr) return false;
-  const bool rests = rests_ > 0;
-  rests_ = rests ? rests_ - 1 : rest_;
-  return !rests;
 }
 
 std::optional<Offsets> LandmarkFollow::find(const cv::Mat& picture, const Pose& pose,
@@ -54,7 +43,6 @@ std::optional<Offsets> LandmarkFollow::by_given(const Pose& pose) const {
 }
 
 void LandmarkFollow::end_picture(const Fit* seen) {
-  if (seen == nullptr) rests_ = 0;
   if (given_ && seen != nullptr && !expression_by_given_.is_calibrated())
     expression_by_given_.calibrate(*given_, seen->pose, seen->offsets);
   given_.reset();

@@ -15,16 +15,12 @@ class LandmarkFollow {
   /// Takes the search's error on this person's resting face as its error always.
   /// @param search  must outlive the object; null: nothing is searched
   /// @param pose    of the head in `first`
-  /// @param rest    Effort::landmark_rest
   LandmarkFollow(const LandmarkSearch* search, const Geometry& geometry, const Pose& pose,
-                 const cv::Mat& first, int rest);
+                 const cv::Mat& first);
 
   /// Sets another tracker's landmarks of the next picture.
   void give(const LandmarkPoints& landmarks) { given_ = landmarks; }
 
-  /// Whether to search the next picture that shows the face; to be asked once for each. Not in `rest`
-  /// pictures after a search while the face is seen: it takes as long as the rest of the tracking.
-  [[nodiscard]] bool is_due();
   /// The most probable offsets by the landmarks of a picture; pupils at rest. Nothing if the landmarks are
   /// not believed.
   /// @param picture  luma, 8 bits
@@ -48,7 +44,6 @@ class LandmarkFollow {
   Geometry geometry_;
   LandmarkExpression expression_, expression_by_given_;
   std::optional<LandmarkPoints> given_;
-  int rest_, rests_ = 0;  ///< pictures in which nothing is searched, and those still to come
 };
 
 }  // namespace fbs

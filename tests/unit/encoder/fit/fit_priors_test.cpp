@@ -10,7 +10,7 @@ namespace {
 cv::Mat1d step_of_priors(const Fit& start, const Fit& fit) {
   const FitColumns columns(kAllParts);
   NormalEquations normal(columns.count());
-  add_priors(columns, start, fit, normal);
+  add_priors(columns, {start}, fit, normal);
   return normal.solve().value();
 }
 

@@ -51,8 +51,34 @@ TEST(PictureFit, TheNearestStartGoesOn) {
     EXPECT_EQ(best.start, near_first ? 0 : 1);
     EXPECT_EQ(best.fit.pose.shift, s.fit.refine(near.fit).pose.shift);
   }
-  const std::array preferred = {FitStart{far.fit, 0.01}, near};
+  const std::array preferred = {FitStart{.fit = far.fit, .counts = 0.01}, near};
   EXPECT_EQ(refined(s.fit, preferred).start, 0);
+}
+
+TEST(PictureFit, LipsAreHeldToTheirStart) {
+  FittedScene s;
+  s.set_picture(s.seen);
+  FitStart start{fit_of(s.seen)};
+  const std::size_t lip = feature(FeatureId::kMouthOuter).first_control;
+  const double before = start.fit.offsets[lip].y += 0.04 * kUnitsPerEyeDistance;
+  const auto moved = [&](double lips) {
+    start.lips = lips;
+    return std::abs(refined(s.fit, {&start, 1}).fit.offsets[lip].y - before);
+  };
+  EXPECT_LT(moved(0.1), 0.5 * moved(1));
+  EXPECT_GT(moved(1), 0);
+}
+
+TEST(PictureFit, AMouthMayOpenWide) {
+  FittedScene s;
+  State truth = s.seen;
+  const Feature& lips = feature(FeatureId::kMouthOuter);
+  for (int c = 0; c < lips.control_count; ++c)
+    truth.control[lips.first_control + c].y += static_cast<int>(0.5 * kUnitsPerEyeDistance);
+  s.set_picture(truth);
+  const Fit found = s.fit.refine(fit_of(truth));
+  for (int c = 0; c < lips.control_count; ++c)
+    EXPECT_GT(found.offsets[lips.first_control + c].y, 0.4 * kUnitsPerEyeDistance);
 }
 
 TEST(PictureFit, PupilsMoveTogether) {

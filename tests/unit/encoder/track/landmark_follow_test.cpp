@@ -37,7 +37,7 @@ class LandmarkFollowTest : public testing::Test {
   TalkerClip clip_{talker_settings(264, 216, 150)};
   AdaptedHead head_ = *adapt_head(clip_.marks(0));
   LandmarkSearch search_{*load_landmarks()};
-  LandmarkFollow follow_{&search_, head_.geometry, head_.pose, view(clip_[0].y), 0};
+  LandmarkFollow follow_{&search_, head_.geometry, head_.pose, view(clip_[0].y)};
 };
 
 TEST_F(LandmarkFollowTest, AFaceAtRestIsAtRest) {
@@ -64,13 +64,6 @@ TEST_F(LandmarkFollowTest, PupilsStayAtRest) {
   ASSERT_TRUE(offsets);
   for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
     EXPECT_EQ((*offsets)[feature(id).first_control], glm::dvec2(0));
-}
-
-TEST_F(LandmarkFollowTest, RestsAfterEachSearch) {
-  LandmarkFollow follow(&search_, head_.geometry, head_.pose, view(clip_[0].y), 2);
-  for (int t = 0; t < 7; ++t) EXPECT_EQ(follow.is_due(), t % 3 == 0) << t;
-  follow.end_picture(nullptr);
-  EXPECT_TRUE(follow.is_due()) << "the face was lost";
 }
 
 TEST_F(LandmarkFollowTest, FindsNothingWhereNoFaceIs) {
