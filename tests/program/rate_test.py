@@ -79,7 +79,7 @@ class Rate(ProgramTest):
             most = max(most, waiting)
         return most
 
-    def stamped(self, header, true, stamp, pictures=75, steady=True):
+    def stamped(self, header, true, stamp, pictures=150, steady=True):
         """Stamps are the clock, in a file and live, whatever the rate in the header of the container.
 
         header   -- the rate in the header
@@ -114,10 +114,10 @@ class Rate(ProgramTest):
         self.stamped(30, 7.5, "TS*4")
 
     def test_stamps_at_three_times_the_rate(self):
-        self.stamped(10, 30, "TS/3", pictures=150)
+        self.stamped(10, 30, "TS/3")
 
     def test_stamps_at_a_third_of_the_rate_for_half_of_the_pictures(self):
-        self.stamped(30, 15, "TS+2*min(N\\,37)/30/TB", steady=False)
+        self.stamped(30, 15, "TS+2*min(N\\,37)/30/TB", pictures=75, steady=False)
 
     def motion(self, source):
         worse = 0
