@@ -94,7 +94,7 @@ class LivePatterns : public PatternPolicy {
   Result<void> code(const Scene& scene, const Plan& plan, SegmentDraft& draft);
   /// Remembers the errors of the segment as sent.
   void learn_errors(const Plan& plan);
-  /// Puts the packets of the previous group before those of this one, if sending them again pays.
+  /// Inserts the packets of the previous group ahead of this group's packets, if sending them again pays.
   void repeat(std::vector<TypedPayload>& packets);
 
   LivePatternSettings settings_;
